@@ -89,8 +89,10 @@ fn comments_can_be_read_alone() {
 
 /// A file without the machine that it is for.
 fn of_any_machine(path: &str) -> String {
-    let machines =
-        ["/unix", "/windows", "/avx2", "/neon", "/arm32", "/arm64", "/s390x", "/unknown", "/wasm", "/x86"];
+    let machines = [
+        "/unix", "/windows", "/avx2", "/neon", "/arm32", "/arm64", "/i686", "/s390x", "/unknown", "/wasm",
+        "/x86_64",
+    ];
     machines.into_iter().fold(path.to_owned(), |path, machine| path.replace(machine, ""))
 }
 

@@ -21,7 +21,7 @@
 //!
 //! Cost: a walk of few steps for each site that was loosened; 20 bytes a site and 4 a cell, where there are weights.
 
-use super::{Delaunay, Geometry, IndexSet};
+use super::{Delaunay, Geometry};
 use crate::complex::Row;
 use crate::error::Result;
 use crate::ids::{SiteId, Slot, VertexId};
@@ -41,9 +41,6 @@ struct Link {
 
 /// How many vertices a change may hide and show so that it knows them.
 const MOST_TURNED: usize = 1024;
-
-/// How many hidden sites are looked at to find out whether one is alone at its place.
-const MOST_LOOKED_AT: usize = 256;
 
 /// Marks indices of sites that are loose. There are fewer sites than this.
 const LOOSE: u32 = 1 << 31;
@@ -69,18 +66,18 @@ pub(super) struct Above {
     all: Vec<SiteId>,
     /// Those that the last insertion has hidden, and a cell that each had before.
     swallowed: Vec<(SiteId, Slot)>,
-    turned: Turned,
+    turned: Turnovers,
 }
 
 /// Vertices that have been hidden, shown, or taken out hidden since a change began, some of them again and again.
 #[derive(Debug, Default)]
-struct Turned {
+struct Turnovers {
     vertices: Vec<VertexId>,
     /// Whether there are no others.
     are_all: bool,
 }
 
-impl Turned {
+impl Turnovers {
     /// A change begins.
     fn begin(&mut self) -> Result<()> {
         self.vertices.clear();
@@ -103,7 +100,7 @@ impl Turned {
 impl Default for Above {
     fn default() -> Self {
         let (links, first, all) = (Vec::new(), Vec::new(), Vec::new());
-        Above { links, first, loose: SiteId::NONE, all, swallowed: Vec::new(), turned: Turned::default() }
+        Above { links, first, loose: SiteId::NONE, all, swallowed: Vec::new(), turned: Turnovers::default() }
     }
 }
 
@@ -140,7 +137,7 @@ impl Above {
             loose: self.loose,
             all: memory::copy_with_room(&self.all, self.links.len())?,
             swallowed: Vec::new(),
-            turned: Turned::default(),
+            turned: Turnovers::default(),
         })
     }
 
@@ -340,29 +337,8 @@ impl<G: Geometry> Delaunay<G> {
     /// The vertices that the last change has hidden, shown, or taken out hidden, some of them again and again; none if
     /// they are too many to be known.
     pub(crate) fn turned(&self) -> Option<&[VertexId]> {
-        let Turned { vertices, are_all } = &self.above.turned;
+        let Turnovers { vertices, are_all } = &self.above.turned;
         are_all.then_some(vertices.as_slice())
-    }
-
-    /// Whether no other site is at the place of a live one, while there are cells and none is loose; `false` as well
-    /// where that would take long to find out.
-    pub(crate) fn is_alone(&mut self, s: SiteId) -> Result<bool> {
-        let place = self.site(s).point;
-        let mut cells = IndexSet::new();
-        if self.is_hidden(s) {
-            let below = self.cell_below(s);
-            if self.corner_at(below, &place).is_some() {
-                return Ok(false);
-            }
-            self.list_cells_at(&place, below, &mut cells)?;
-        } else {
-            self.gather_star(s)?;
-        }
-        let around = self.star.iter().map(|&(cell, _)| cell).filter(|_| cells.as_slice().is_empty());
-        let mut there =
-            around.chain(cells.as_slice().iter().copied()).flat_map(|cell| self.sites_above(cell));
-        let is_other = |other: SiteId| other != s && self.site(other).point.as_ref() == place.as_ref();
-        Ok(!there.by_ref().take(MOST_LOOKED_AT).any(is_other) && there.next().is_none())
     }
 
     /// Takes a hidden site out of its list, if it is in one.

@@ -2,9 +2,12 @@
 
 use super::cavity::Cavity;
 use super::geometry::Insert;
-use super::{Delaunay, Geometry};
+use super::{Delaunay, Geometry, IndexSet};
 use crate::error::Result;
 use crate::ids::{SiteId, Slot};
+
+/// How many hidden sites are looked at to find out whether one is alone at its place.
+const MOST_LOOKED_AT: usize = 256;
 
 impl<G: Geometry> Delaunay<G> {
     /// The cell below a hidden site.
@@ -25,6 +28,27 @@ impl<G: Geometry> Delaunay<G> {
         self.gather_star(s)?;
         self.loosen_star();
         Ok(())
+    }
+
+    /// Whether no other site is at the place of a live one, while there are cells and none is loose; `false` as well
+    /// where that would take long to find out.
+    pub(crate) fn is_alone(&mut self, s: SiteId) -> Result<bool> {
+        let place = self.site(s).point;
+        let mut cells = IndexSet::new();
+        if self.is_hidden(s) {
+            let below = self.cell_below(s);
+            if self.corner_at(below, &place).is_some() {
+                return Ok(false);
+            }
+            self.list_cells_at(&place, below, &mut cells)?;
+        } else {
+            self.gather_star(s)?;
+        }
+        let around = self.star.iter().map(|&(cell, _)| cell).filter(|_| cells.as_slice().is_empty());
+        let mut there =
+            around.chain(cells.as_slice().iter().copied()).flat_map(|cell| self.sites_above(cell));
+        let is_other = |other: SiteId| other != s && self.site(other).point.as_ref() == place.as_ref();
+        Ok(!there.by_ref().take(MOST_LOOKED_AT).any(is_other) && there.next().is_none())
     }
 
     /// How many sites are loose.
