@@ -32,6 +32,7 @@ add_custom_command(OUTPUT ${made}
           "-DSTRIP=${CMAKE_STRIP}" "-DLINKER=${CMAKE_LINKER}" "-DOBJCOPY=${CMAKE_OBJCOPY}" "-DAR=${CMAKE_AR}"
           -P "${CMAKE_CURRENT_LIST_DIR}/${strip}.cmake"
   DEPENDS ${names} ${headers} "${CMAKE_CURRENT_LIST_DIR}/${strip}.cmake" "${CMAKE_CURRENT_LIST_DIR}/functions.cmake"
+    "${CMAKE_CURRENT_LIST_DIR}/run.cmake"
   COMMENT "Stripping the libraries" VERBATIM)
 add_custom_target(deldrift_stripped ALL DEPENDS ${made})
 

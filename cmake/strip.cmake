@@ -1,13 +1,7 @@
 # The libraries in FROM, without debug information, to TO. The static one becomes a single object in which only what the
 # headers in the folder HEADERS declare is global: the rest is of no use to programs, and could clash with another
 # library written in Rust.
-function(run)
-  execute_process(COMMAND ${ARGV} RESULT_VARIABLE result)
-  if(result)
-    message(FATAL_ERROR "${ARGV}: ${result}")
-  endif()
-endfunction()
-
+include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/functions.cmake")
 
 file(MAKE_DIRECTORY "${TO}")

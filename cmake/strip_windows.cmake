@@ -1,12 +1,6 @@
 # The libraries for Windows in FROM, without debug information, to TO, and the list of the functions that the DLL exports,
 # those that the headers in the folder HEADERS declare, of which other compilers make an import library.
-function(run)
-  execute_process(COMMAND ${ARGV} RESULT_VARIABLE result)
-  if(result)
-    message(FATAL_ERROR "${ARGV}: ${result}")
-  endif()
-endfunction()
-
+include("${CMAKE_CURRENT_LIST_DIR}/run.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/functions.cmake")
 
 file(MAKE_DIRECTORY "${TO}")

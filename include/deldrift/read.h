@@ -415,7 +415,7 @@ deldrift_status deldrift_conflicts(const deldrift_triangulation *t,
 /// then that are corners.
 ///
 /// Cost: for each box that of deldrift_locate, and the cells and hull facets in its reach, whether in the mask or not;
-/// k log k for the k cells told.
+/// k log k for the k cells told. With weights n as well, once.
 ///
 /// Errors: DELDRIFT_SIZE_OVERFLOW, DELDRIFT_WRONG_COUNT for a mask of another length, DELDRIFT_INVALID_VALUE for NaN,
 /// DELDRIFT_OUT_OF_MEMORY.

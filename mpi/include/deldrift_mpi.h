@@ -240,7 +240,7 @@ deldrift_status deldrift_mpi_stage_insertions(deldrift_mpi *m, const double *pos
 /// Cost: count, in the mean over many calls.
 ///
 /// Errors: those of deldrift_mpi_stage_insertions, also for a weight; DELDRIFT_NOT_WEIGHTED.
-deldrift_status deldrift_mpi_stage_weighted_insertions(deldrift_mpi *m, const double *positions,
+deldrift_status deldrift_mpi_stage_insertions_with_weights(deldrift_mpi *m, const double *positions,
                                                        const double *weights, const uint64_t *ids, size_t count);
 
 /// Stages the removal of count own vertices by the next commit: all, or none if it fails.

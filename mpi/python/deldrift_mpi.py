@@ -108,7 +108,7 @@ def _load() -> ctypes.CDLL:
         "cell_shifts": [pointer, pointer, size, count],
         "periods": [pointer, pointer, size, count],
         "stage_insertions": [pointer, pointer, pointer, size],
-        "stage_weighted_insertions": [pointer, pointer, pointer, pointer, size],
+        "stage_insertions_with_weights": [pointer, pointer, pointer, pointer, size],
         "stage_removals": [pointer, pointer, size],
         "discard": [pointer],
         "commit": [pointer, pointer, size, POINTER(Report)],
@@ -416,7 +416,7 @@ class Delaunay:
             if weights.shape != ids.shape:
                 raise ValueError(f"weights has the shape {weights.shape}, and there are {len(ids)} ids")
             given = (_address(points), _address(weights), _address(ids), len(ids))
-            _check(_library.deldrift_mpi_stage_weighted_insertions(self._handle, *given), False)
+            _check(_library.deldrift_mpi_stage_insertions_with_weights(self._handle, *given), False)
             return
         _check(
             _library.deldrift_mpi_stage_insertions(self._handle, _address(points), _address(ids), len(ids)), False

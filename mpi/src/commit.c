@@ -54,7 +54,7 @@ static void refuse_without_weights(const deldrift_mpi *m, dm_refusal *refusal) {
         dm_refuse(refusal, DELDRIFT_NOT_WEIGHTED, "m has no weights, and this function is for those that have");
 }
 
-deldrift_status deldrift_mpi_stage_weighted_insertions(deldrift_mpi *m, const double *positions,
+deldrift_status deldrift_mpi_stage_insertions_with_weights(deldrift_mpi *m, const double *positions,
                                                        const double *weights, const uint64_t *ids, size_t count) {
     if (!m) return dm_no_handle();
     dm_refusal refusal = {DELDRIFT_OK, ""};

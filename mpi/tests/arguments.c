@@ -149,7 +149,7 @@ static void weights_are_checked(deldrift_mpi *plain, const double *points) {
     REFUSED(deldrift_mpi_commit_weighted(m, points, weights, is_wrong ? 3 : 4, NULL), DELDRIFT_WRONG_COUNT, who);
     REFUSED(deldrift_mpi_commit_weighted(m, NULL, NULL, is_wrong ? 4 : 0, NULL), DELDRIFT_NULL_ARGUMENT, who);
     double place[2] = {0.5, 0.5}, heavy = NAN;
-    CHECK(deldrift_mpi_stage_weighted_insertions(m, place, &heavy, ids, 1) == DELDRIFT_NOT_FINITE);
+    CHECK(deldrift_mpi_stage_insertions_with_weights(m, place, &heavy, ids, 1) == DELDRIFT_NOT_FINITE);
     OK(deldrift_mpi_timestamp(m, &after));
     CHECK(number == after);
     OK(deldrift_mpi_commit_weighted(m, points, weights, 4, NULL));
@@ -160,9 +160,9 @@ static void weights_are_checked(deldrift_mpi *plain, const double *points) {
         CHECK(report.messages == 0 && report.collectives == 1);
     }
     deldrift_mpi_destroy(m);
-    CHECK(deldrift_mpi_stage_weighted_insertions(NULL, place, NULL, ids, 1) == DELDRIFT_NULL_ARGUMENT);
+    CHECK(deldrift_mpi_stage_insertions_with_weights(NULL, place, NULL, ids, 1) == DELDRIFT_NULL_ARGUMENT);
     CHECK(deldrift_mpi_commit_weighted(NULL, place, NULL, 1, NULL) == DELDRIFT_NULL_ARGUMENT);
-    CHECK(deldrift_mpi_stage_weighted_insertions(plain, place, NULL, ids, 1) == DELDRIFT_NOT_WEIGHTED);
+    CHECK(deldrift_mpi_stage_insertions_with_weights(plain, place, NULL, ids, 1) == DELDRIFT_NOT_WEIGHTED);
     CHECK(deldrift_mpi_commit_weighted(plain, points, weights, 4, NULL) == DELDRIFT_NOT_WEIGHTED);
 }
 

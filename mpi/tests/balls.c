@@ -32,7 +32,8 @@ int main(int argc, char **argv) {
         }
         // Own vertices are hidden here exactly if they are so in the triangulation of all.
         const deldrift_triangulation *t;
-        size_t n = 0, ids = 0, count = COUNT, hidden[2] = {0, 0};
+        size_t n = 0, ids = 0, count = COUNT;
+        uint64_t hidden[2] = {0, 0};
         uint32_t vertices[COUNT];
         deldrift_mpi_local(m, &t);
         deldrift_hidden_by_weight(t, NULL, NULL, 0, &n);
@@ -47,7 +48,7 @@ int main(int argc, char **argv) {
         free(is_hidden);
         MPI_Reduce(&hidden[0], &hidden[1], 1, MPI_UINT64_T, MPI_SUM, 0, MPI_COMM_WORLD);
         if (rank == 0 && step % 4 == 0)
-            printf("radii up to %.2f: %zu of %d balls are hidden\n", scale, hidden[1], size * COUNT);
+            printf("radii up to %.2f: %lu of %d balls are hidden\n", scale, (unsigned long)hidden[1], size * COUNT);
     }
     free(centres);
     deldrift_mpi_destroy(m);

@@ -158,7 +158,7 @@ static void refuse_memory(uint32_t d, bool is_weighted, int who, size_t *refused
         double *weights = malloc((count + 1) * sizeof *weights);
         for (size_t i = 0; i < count * d; i++) far[i] = random_number(&state);
         for (size_t i = 0; i <= count; i++) weights[i] = 0.02 * random_number(&state);
-        OK(is_weighted ? deldrift_mpi_stage_weighted_insertions(m, place, weights, &id, 1)
+        OK(is_weighted ? deldrift_mpi_stage_insertions_with_weights(m, place, weights, &id, 1)
                        : deldrift_mpi_stage_insertions(m, place, &id, 1));
         if (count) OK(deldrift_mpi_stage_removals(m, &first, 1));
         OK(deldrift_mpi_timestamp(m, &before));

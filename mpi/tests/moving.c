@@ -86,7 +86,7 @@ static void stage_edits(history *h) {
     double weights[20];
     for (size_t k = 0; k < insertions; k++) weights[k] = any_weight(h, k % 2);
     if (h->heaviest > 0 && insertions % 4)
-        OK(deldrift_mpi_stage_weighted_insertions(h->m, places, weights, ids, insertions));
+        OK(deldrift_mpi_stage_insertions_with_weights(h->m, places, weights, ids, insertions));
     else
         OK(deldrift_mpi_stage_insertions(h->m, places, ids, insertions));
     uint32_t *removed = malloc((h->count + 1) * sizeof *removed);

@@ -44,7 +44,7 @@ static void stage_edits(history *h) {
     }
     if (h->heaviest > 0) {
         double *weights = make_weights(h, insertions);
-        OK(deldrift_mpi_stage_weighted_insertions(h->m, places, weights, ids, insertions));
+        OK(deldrift_mpi_stage_insertions_with_weights(h->m, places, weights, ids, insertions));
         free(weights);
     } else {
         OK(deldrift_mpi_stage_insertions(h->m, places, ids, insertions));
@@ -268,7 +268,7 @@ static void refuse_memory(uint32_t d, double heaviest, long *refused) {
         for (size_t i = 0; i < h.count * d; i++) far[i] = h.positions[i] + random_number(&h.state);
         place(&h, &h.state, inserted);
         double *weights = make_weights(&h, h.count + 1);
-        OK(heaviest > 0 ? deldrift_mpi_stage_weighted_insertions(h.m, inserted, weights + h.count, &id, 1)
+        OK(heaviest > 0 ? deldrift_mpi_stage_insertions_with_weights(h.m, inserted, weights + h.count, &id, 1)
                         : deldrift_mpi_stage_insertions(h.m, inserted, &id, 1));
         if (h.count) OK(deldrift_mpi_stage_removals(h.m, &first, 1));
         OK(deldrift_mpi_timestamp(h.m, &before));

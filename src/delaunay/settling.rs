@@ -43,10 +43,9 @@ impl<G: Geometry> Delaunay<G> {
             self.list_cells_at(&place, below, &mut cells)?;
         } else {
             self.gather_star(s)?;
+            self.star.iter().try_for_each(|&(cell, _)| cells.insert(cell).map(drop))?;
         }
-        let around = self.star.iter().map(|&(cell, _)| cell).filter(|_| cells.as_slice().is_empty());
-        let mut there =
-            around.chain(cells.as_slice().iter().copied()).flat_map(|cell| self.sites_above(cell));
+        let mut there = cells.as_slice().iter().flat_map(|&cell| self.sites_above(cell));
         let is_other = |other: SiteId| other != s && self.site(other).point.as_ref() == place.as_ref();
         Ok(!there.by_ref().take(MOST_LOOKED_AT).any(is_other) && there.next().is_none())
     }
